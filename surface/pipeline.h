@@ -80,7 +80,7 @@ class Pipeline {
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
   bool is_right_within(const SurfaceMesh& mesh, double error);
   void decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses, double share);
-  void improve_within_promise(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
+  void improve_within_promise(SurfaceMesh& mesh, std::span<const Vec3> witnesses, KnownTriangles left = {});
   [[nodiscard]] bool is_compared() const;
   void look_in_world(SurfaceMesh& mesh);
   void uncross_by_steps(SurfaceMesh& mesh);

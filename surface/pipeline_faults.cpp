@@ -143,6 +143,7 @@ MeshFaults Pipeline::shaped_cubes(SurfaceMesh& mesh) {
   constexpr int kMostTimes = 3;
   merge_in_world(mesh);
   const ShapeStats shape_before = result_.shape;
+  const KnownTriangles left_before = left_bad_;
   Observer* const observer = controls_.observer();
   controls_.set_observer(nullptr);  // the mesh may be taken back
   std::optional<MeshFaults> unshaped;
@@ -153,7 +154,7 @@ MeshFaults Pipeline::shaped_cubes(SurfaceMesh& mesh) {
     if (time == 0) {
       improve(shaped, parameters_.shape.rounds);
     } else {
-      improve_within_promise(shaped, missed);
+      improve_within_promise(shaped, missed, left_before);
     }
     merge_in_world(shaped);
     faults = faults_of(shaped);

@@ -234,12 +234,12 @@ Promise Pipeline::stated() const {
 
 // Better angles for what the other steps would take too far: where steps had brought triangles near, and in what comes
 // from cubes. Decimation makes no angle smaller than it was; with fewer vertices these have room to get better.
-void Pipeline::improve_within_promise(SurfaceMesh& mesh, std::span<const Vec3> witnesses) {
+// `left`: triangles that are left alone.
+void Pipeline::improve_within_promise(SurfaceMesh& mesh, std::span<const Vec3> witnesses, KnownTriangles left) {
   if (!improves_shape(parameters_) || controls_.stopped()) return;
   ShapeOptions options = shape_options(parameters_);
   options.max_height = options.max_distance = options.max_sample = promise_.max_distance;
   options.witnesses.assign(witnesses.begin(), witnesses.end());
-  KnownTriangles left;
   timed(result_.shape, [&] { improve_shape(mesh, *surface_, options, controls_, result_.shape, left); });
 }
 

@@ -35,7 +35,7 @@ void PatchImprovement::search_on(int turns, double goal) {
   guard_.set_freedom(kFreedom);
   const double whole_goal = std::exchange(goal_, goal);
   for (int turn = 0; turn < turns; ++turn) {
-    const std::vector<std::uint32_t> bad = patch_.triangles_below(goal_);
+    const std::vector<std::uint32_t> bad = bad_triangles(goal_);
     if (bad.empty()) break;
     Rng random(static_cast<std::uint64_t>(turn));
     for (const std::uint32_t t : bad) {
@@ -44,12 +44,9 @@ void PatchImprovement::search_on(int turns, double goal) {
     }
   }
   goal_ = whole_goal;
-  // With a lower goal, what is just above it may have been added.
-  if (goal < goal_) run(patch_.triangles_below(goal_), kFreedom, 1);
 }
 
 void PatchImprovement::search_around(std::uint32_t triangle, int turn, Rng& random) {
-  const BadLeft before = bad_left();
   const std::size_t steps_before = patch_.steps(), first_added = patch_.triangle_count();
   const auto counted = stats_.steps;
   disturb(triangle, turn % kWideTurns == kWideTurns - 1, random);
@@ -67,20 +64,23 @@ void PatchImprovement::search_around(std::uint32_t triangle, int turn, Rng& rand
     goal_ = goal;
   }
   run(added_below(goal_), kFreedom, turn % kDeepTurns == kDeepTurns - 1 ? kDepth : 1);
-  const BadLeft now = bad_left();
+  BadLeft before, now;
+  for (const std::uint32_t t : patch_.removed_since(steps_before)) {
+    if (t < first_added) before.add(patch_.quality(t), goal_);
+  }
+  for (auto t = static_cast<std::uint32_t>(first_added); t < patch_.triangle_count(); ++t) {
+    if (patch_.has(t)) now.add(patch_.quality(t), goal_);
+  }
   if (now.count < before.count || (now.count == before.count && now.logarithms >= before.logarithms)) return;
   while (patch_.steps() > steps_before) patch_.undo();
   stats_.steps = counted;
 }
 
-PatchImprovement::BadLeft PatchImprovement::bad_left() const {
-  constexpr double kLeast = 1e-6;  // quality of one that is too far
-  BadLeft left;
-  for (const std::uint32_t t : patch_.triangles_below(goal_)) {
-    ++left.count;
-    left.logarithms += std::log(std::max(patch_.quality(t), kLeast) / goal_);
-  }
-  return left;
+void PatchImprovement::BadLeft::add(double quality, double goal) {
+  constexpr double kLeast = 1e-6;  // of one that is too far
+  if (quality >= goal) return;
+  ++count;
+  logarithms += std::log(std::max(quality, kLeast) / goal);
 }
 
 // Steps at random at the triangles that share a corner with a bad one; with `is_wide` also with bad ones among these.

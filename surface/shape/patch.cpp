@@ -116,14 +116,6 @@ bool Patch::find_link(std::uint32_t v, VertexLink& link) const {
          (!link.is_closed || star.size() >= 3);
 }
 
-std::vector<std::uint32_t> Patch::triangles_below(double quality) const {
-  std::vector<std::uint32_t> below;
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    if (has(t) && qualities_[t] < quality) below.push_back(t);
-  }
-  return below;
-}
-
 std::vector<std::uint32_t> Patch::removed_since(std::size_t steps) const {
   std::vector<std::uint32_t> removed;
   for (std::size_t i = steps; i < journal_.size(); ++i) {

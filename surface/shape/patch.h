@@ -76,9 +76,6 @@ class Patch {
   // the same time (but not is_whole()).
   bool find_link(std::uint32_t v, VertexLink& link) const;
 
-  // The triangles of a quality below a bound.
-  [[nodiscard]] std::vector<std::uint32_t> triangles_below(double quality) const;
-
   void apply(const PatchStep& step);
   // Takes back the latest step that was applied.
   void undo();

@@ -15,16 +15,28 @@ void sort_best_first(std::vector<PatchStep>& steps) {
 
 }  // namespace
 
-PatchImprovement::PatchImprovement(Patch& patch, const PatchPlan& plan, const Isosurface& isosurface,
+PatchImprovement::PatchImprovement(NumberedPatch& patch, const PatchPlan& plan, const Isosurface& isosurface,
                                    const ShapeOptions& options, Controls controls, ShapeStats& stats)
-    : patch_(patch),
+    : patch_(patch.patch),
+      given_(patch.bad),
+      first_added_(static_cast<std::uint32_t>(patch_.triangle_count())),
       room_(plan.room),
-      several_in_all_(kSeveralRounds * kMostSeveral + patch.triangle_count() / kTrianglesPerSeveral),
+      several_in_all_(kSeveralRounds * kMostSeveral + patch_.triangle_count() / kTrianglesPerSeveral),
       goal_(std::sin(options.min_angle)),
-      guard_(patch, plan.crossings, isosurface, options, stats.search),
+      guard_(patch_, plan.crossings, isosurface, options, stats.search),
       controls_(std::move(controls)),
       stats_(stats),
-      steps_(patch, isosurface, stats.search) {}
+      steps_(patch_, isosurface, stats.search) {}
+
+std::vector<std::uint32_t> PatchImprovement::bad_triangles(double goal) const {
+  std::vector<std::uint32_t> bad;
+  const auto add_bad = [&](std::uint32_t t) {
+    if (patch_.has(t) && patch_.quality(t) < goal) bad.push_back(t);
+  };
+  for (const std::uint32_t t : given_) add_bad(t);
+  for (std::uint32_t t = first_added_; t < patch_.triangle_count(); ++t) add_bad(t);
+  return bad;
+}
 
 void PatchImprovement::run(std::span<const std::uint32_t> bad, double freedom, int depth) {
   guard_.set_freedom(freedom);

@@ -21,8 +21,12 @@ namespace deliso {
 class PatchImprovement {
  public:
   // A step's triangles, old and new, lie within one of the plan's boxes.
-  PatchImprovement(Patch& patch, const PatchPlan& plan, const Isosurface& isosurface, const ShapeOptions& options,
-                   Controls controls, ShapeStats& stats);
+  PatchImprovement(NumberedPatch& patch, const PatchPlan& plan, const Isosurface& isosurface,
+                   const ShapeOptions& options, Controls controls, ShapeStats& stats);
+
+  // The triangles below a goal: of those given with the patch, and of those added since. (Other bad ones in it belong
+  // to other passes, where they have been or will be tried.)
+  [[nodiscard]] std::vector<std::uint32_t> bad_triangles(double goal) const;
 
   // Improves the given triangles as long as steps are found. Each improves the worst of what it replaces and adds no
   // more than one bad triangle beyond those that it removes. `freedom`: by this factor steps may leave the isosurface
@@ -69,12 +73,12 @@ class PatchImprovement {
   [[nodiscard]] std::size_t count_bad(std::span<const std::uint32_t> triangles) const;
   [[nodiscard]] std::size_t bad_added(std::size_t first_added) const;
   [[nodiscard]] std::uint32_t worst_added(std::size_t first_added) const;
-  // All triangles below the goal: how many, and their qualities, in goals. As logarithms, for the worst count most.
+  // Triangles below the goal: how many, and their qualities, in goals. As logarithms, for the worst count most.
   struct BadLeft {
     std::size_t count = 0;
     double logarithms = 0;  // their sum
+    void add(double quality, double goal);
   };
-  [[nodiscard]] BadLeft bad_left() const;
   void search_around(std::uint32_t triangle, int turn, Rng& random);
   void disturb(std::uint32_t triangle, bool is_wide, Rng& random);
   void try_refinement(std::uint32_t triangle, std::vector<std::uint32_t>& tried);
@@ -90,6 +94,8 @@ class PatchImprovement {
   void queue_added(std::size_t first);
 
   Patch& patch_;
+  const std::vector<std::uint32_t> given_;
+  const std::uint32_t first_added_;  // triangle, by a step
   const BoxSet& room_;
   bool is_refining_ = false, may_be_far_ = false;
   int depth_ = 1;

@@ -20,6 +20,9 @@ constexpr int kMostDepth = 3;        // of steps that are tried together
 constexpr double kMostFreedom = 16;  // to leave the isosurface (patch_improvement.h)
 constexpr std::size_t kMostWorst = 10;
 constexpr std::size_t kMostBoxes = 1000;  // of a patch that is worked on as a whole
+// The first rounds are for all bad triangles, those after them, which take ten times as long for each, for so many.
+constexpr int kShallowRounds = 2;
+constexpr std::size_t kDeepAtLeast = 1000, kTrianglesPerDeep = 500;
 
 std::vector<std::uint32_t> bad_triangles(const SurfaceMesh& mesh, double goal, int threads) {
   return collect_in_blocks<std::uint32_t>(
@@ -31,26 +34,30 @@ std::vector<std::uint32_t> bad_triangles(const SurfaceMesh& mesh, double goal, i
       });
 }
 
-// Steps first; then refinements, one after the other freer to leave the isosurface.
-void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double goal, int rounds) {
-  for (int round = 0; round < rounds && !patch.bad.empty(); ++round) {
-    improvement.run(patch.bad, std::ldexp(2.0, round), std::min(round + 1, kMostDepth));
-    patch.bad = patch.patch.triangles_below(goal);
+// Rounds of steps from `first` to before `end`, each freer to leave the isosurface.
+void improve_by_steps(PatchImprovement& improvement, double goal, int first, int end) {
+  std::vector<std::uint32_t> bad = improvement.bad_triangles(goal);
+  for (int round = first; round < end && !bad.empty(); ++round) {
+    improvement.run(bad, std::ldexp(2.0, round), std::min(round + 1, kMostDepth));
+    bad = improvement.bad_triangles(goal);
   }
-  if (rounds < kMostDepth) return;
+}
+
+// Refinements, one after the other freer to leave the isosurface.
+void improve_by_refinement(PatchImprovement& improvement, double goal) {
   struct Refinement {
     double freedom;
     bool may_be_far;
   };
   for (const auto& [freedom, may_be_far] : {Refinement{4, false}, {kMostFreedom, false}, {kMostFreedom, true}}) {
-    if (patch.bad.empty()) return;
-    improvement.refine_around(patch.bad, freedom, may_be_far);
-    patch.bad = patch.patch.triangles_below(goal);
+    const std::vector<std::uint32_t> bad = improvement.bad_triangles(goal);
+    if (bad.empty()) return;
+    improvement.refine_around(bad, freedom, may_be_far);
   }
 }
 
 // Turns of iterated search for each of so many bad triangles of a mesh: no fewer than these, or none.
-constexpr std::size_t kFewestTurns = 25;
+constexpr std::size_t kFewestTurns = 60;
 constexpr std::size_t kTrianglesPerTurn = 50, kTurnsAtLeast = 400;  // of all bad triangles together
 
 int turns_of_search(std::size_t bad, std::size_t triangles) {
@@ -60,12 +67,11 @@ int turns_of_search(std::size_t bad, std::size_t triangles) {
   return turns < kFewestTurns ? 0 : static_cast<int>(turns);
 }
 
-// The goal that is missed by no more triangles than can be searched for. Masks and labels have one bad triangle in a
-// few hundred: for all of them it would take longer than all else, for the worst of them it does not.
-double goal_of_search(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double goal) {
+// The goal that is missed by no more than `most` triangles. Masks and labels have one bad triangle in a few hundred:
+// for all of them deep search would take longer than all else, for the worst of them it does not.
+double lowered_goal(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double goal, std::size_t most) {
   // Of a sine: its square, which is compared, may be rounded to more than that of the same triangle.
   constexpr double kJustBelow = 1 - 1e-12;
-  const std::size_t most = (kTurnsAtLeast + mesh.triangles.size() / kTrianglesPerTurn) / kFewestTurns;
   if (bad.size() <= most) return goal;
   std::vector<double> sines;
   sines.reserve(bad.size());
@@ -78,57 +84,49 @@ double goal_of_search(const SurfaceMesh& mesh, std::span<const std::uint32_t> ba
   return kJustBelow * *first_without;
 }
 
-void forget_known(const SurfaceMesh& mesh, const KnownTriangles& known, std::vector<std::uint32_t>& triangles) {
-  std::erase_if(triangles, [&](std::uint32_t t) { return known.has(mesh, t); });
-}
-
-// Has the patches of each pass worked on: work(patch, plan, counted).
-template <class Work>
-void work_in_passes(SurfaceMesh& mesh, std::vector<std::uint32_t> bad, const KnownTriangles& left,
-                    const ExactSurface& surface, double goal, Controls& controls, ShapeStats& stats, const Work& work) {
-  const PatchBoxes boxes(mesh, bad, kReach, kMostBoxes);
-  for (std::size_t pass = 0; pass < boxes.passes().size() && !controls.poll(); ++pass) {
-    if (pass > 0) {
-      bad = bad_triangles(mesh, goal, surface.threads);
-      forget_known(mesh, left, bad);
-    }
-    controls.report("shape", mesh.points.size(), bad.size());
-    work_in_patches(mesh, plan_pass(mesh, bad, boxes, pass, surface), surface.threads, stats, work);
-  }
-}
-
 }  // namespace
 
 void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOptions& options, Controls& controls,
                    ShapeStats& stats, KnownTriangles& left) {
-  double goal = std::sin(options.min_angle);
-  std::vector<std::uint32_t> bad = bad_triangles(mesh, goal, surface.threads);
-  forget_known(mesh, left, bad);
-  stats.bad_before += static_cast<std::int64_t>(bad.size());
-  const auto improve = [&](int rounds, int turns) {
-    work_in_passes(mesh, bad, left, surface, goal, controls, stats,
-                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
-                     PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
-                                                  controls.for_part(1, mesh.points.size()), part);
-                     improve_patch(patch, improvement, goal, rounds);
-                     improvement.search_on(turns, goal);
-                   });
+  const double goal = std::sin(options.min_angle);
+  const auto bad_now = [&](double below) {
+    std::vector<std::uint32_t> bad = bad_triangles(mesh, below, surface.threads);
+    std::erase_if(bad, [&](std::uint32_t t) { return left.has(mesh, t); });
+    return bad;
   };
-  improve(options.rounds, 0);
-  if (options.rounds < kMostDepth || controls.poll()) return;
-  // What these have left is searched for on its own, in smaller patches.
-  bad = bad_triangles(mesh, goal, surface.threads);
-  forget_known(mesh, left, bad);
-  const double lower = goal_of_search(mesh, bad, goal);
-  if (lower < goal) {
-    bad = bad_triangles(mesh, lower, surface.threads);
-    forget_known(mesh, left, bad);
-  }
-  goal = lower;
-  const int turns = turns_of_search(bad.size(), mesh.triangles.size());
-  if (turns > 0) improve(0, turns);
+  std::vector<std::uint32_t> bad = bad_now(goal);
+  stats.bad_before += std::ssize(bad);
+  // Each phase works on so many of the worst of what those before have left, in patches of their own.
+  const auto improve = [&](std::size_t most, const auto& work) {
+    if (bad.empty() || controls.poll()) return;
+    const double lower = lowered_goal(mesh, bad, goal, most);
+    if (lower < goal) bad = bad_now(lower);
+    const PatchBoxes boxes(mesh, bad, kReach, kMostBoxes);
+    for (std::size_t pass = 0; pass < boxes.passes().size() && !controls.poll(); ++pass) {
+      if (pass > 0) bad = bad_now(lower);
+      controls.report("shape", mesh.points.size(), bad.size());
+      work_in_patches(mesh, plan_pass(mesh, bad, boxes, pass, surface), surface.threads, stats,
+                      [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
+                        PatchImprovement improvement(patch, plan, surface.isosurface, options,
+                                                     controls.for_part(1, mesh.points.size()), part);
+                        work(improvement, lower);
+                      });
+    }
+    bad = bad_now(goal);
+  };
+  const std::size_t triangles = mesh.triangles.size();
+  const int shallow = std::min(options.rounds, kShallowRounds);
+  improve(triangles, [&](auto& patch, double below) { improve_by_steps(patch, below, 0, shallow); });
+  improve(kDeepAtLeast + triangles / kTrianglesPerDeep, [&](auto& patch, double below) {
+    improve_by_steps(patch, below, shallow, options.rounds);
+    if (options.rounds >= kMostDepth) improve_by_refinement(patch, below);
+  });
+  if (options.rounds < kMostDepth) return;
+  const std::size_t searched = std::min(bad.size(), (kTurnsAtLeast + triangles / kTrianglesPerTurn) / kFewestTurns);
+  const int turns = turns_of_search(searched, triangles);
+  if (turns > 0) improve(searched, [&](auto& patch, double below) { patch.search_on(turns, below); });
   if (controls.poll()) return;
-  for (const std::uint32_t t : bad_triangles(mesh, std::sin(options.min_angle), surface.threads)) left.add(mesh, t);
+  for (const std::uint32_t t : bad) left.add(mesh, t);
 }
 
 void count_bad_triangles(const SurfaceMesh& mesh, const ShapeOptions& options, int threads, ShapeStats& stats) {
@@ -152,12 +150,13 @@ void replace_wrong_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> w
   work_in_patches(mesh, plans, surface.threads, stats,
                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
                     for (const std::uint32_t t : patch.bad) patch.patch.spoil(t);
-                    PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
+                    PatchImprovement improvement(patch, plan, surface.isosurface, options,
                                                  controls.for_part(1, mesh.points.size()), part);
-                    improve_patch(patch, improvement, goal, options.rounds);
-                    // The search is for all that are bad in a patch, on masks many more than are wrong. The turns are
-                    // shared as if the other patches had as many.
-                    improvement.search_on(turns_of_search(plans.size() * patch.bad.size(), triangles), goal);
+                    improve_by_steps(improvement, goal, 0, options.rounds);
+                    if (options.rounds >= kMostDepth) improve_by_refinement(improvement, goal);
+                    // The turns are shared as if the other patches had as many left.
+                    const std::size_t left = plans.size() * improvement.bad_triangles(goal).size();
+                    improvement.search_on(turns_of_search(left, triangles), goal);
                   });
 }
 
