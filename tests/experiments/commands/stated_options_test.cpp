@@ -1,0 +1,105 @@
+// An option and --set that state one parameter, and two of --set.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/support/program_runner.h"
+
+namespace deliso::testing {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+// All of this is found before the volume is looked for.
+ProgramResult mesh(const Arguments& more) {
+  Arguments arguments = {"mesh", "no.nrrd", "--isovalue", "0.5", "-o", "x.ply"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_deliso(arguments);
+}
+
+bool is_of_the_volume(const ProgramResult& result) { return result.err.find("no.nrrd") != std::string::npos; }
+
+struct Pair {
+  Arguments option;
+  std::string key, same, other;
+};
+
+const std::vector<Pair>& pairs() {
+  static const std::vector<Pair> all = {
+      {{"--closed"}, "boundary", "closed", "open"},
+      {{"--label", "5"}, "field.label", "5", "-7"},
+      {{"--label", "5,6"}, "field.label", "null", "5"},
+      {{"--smooth", "1.5"}, "field.smooth", "1.50", "2"},
+      {{"--smooth", "0"}, "field.smooth", "null", "2"},
+      {{"--invert"}, "field.invert", "true", "false"},
+      {{"--max-error", "0.5"}, "size.max_error", ".5", "0.25"},
+      {{"--max-edge", "2"}, "size.max_edge", "2", "null"},
+      {{"--min-angle", "20"}, "size.min_angle", "20", "25"},
+      {{"--max-aspect", "5"}, "size.max_aspect", "5.0", "6"},
+      {{"--target-vertices", "300"}, "size.target_vertices", "3e2", "301"},
+      {{"--keep-largest", "1"}, "components.keep_largest", "1", "2"},
+      {{"--min-component", "50"}, "components.min_vertices", "50", "5"},
+      {{"--min-component", "area:2.5"}, "components.min_area", "2.5", "3"},
+      {{"--min-component", "volume:10"}, "components.min_volume", "10", "3"},
+      {{"--fill-cavities"}, "components.fill_cavities", "true", "false"},
+      {{"--region", "1:5,2:6,3:7"}, "region.i0", "1", "0"},
+      {{"--region", "1:5,2:6,3:7"}, "region.k1", "7", "8"},
+  };
+  return all;
+}
+
+TEST(StatedOptions, AnOptionAndSetThatDisagreeAreRefused) {
+  for (const Pair& pair : pairs()) {
+    const std::string typed = pair.option.front() + (pair.option.size() > 1 ? " " + pair.option.back() : "");
+    SCOPED_TRACE(typed);
+    Arguments arguments = pair.option;
+    arguments.insert(arguments.end(), {"--set", pair.key + "=" + pair.other});
+    const ProgramResult refused = mesh(arguments);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.err, "deliso: " + typed + ": states another " + pair.key + " than --set " + pair.key + "=" +
+                               pair.other + ", expected one value; leave one of the two out\n");
+    arguments.back() = pair.key + "=" + pair.same;
+    const ProgramResult taken = mesh(arguments);
+    EXPECT_TRUE(is_of_the_volume(taken)) << taken.err;
+  }
+}
+
+TEST(StatedOptions, AssignmentsThatDisagreeAreRefused) {
+  const std::string expected =
+      "deliso: --set certify=true: states another certify than --set certify=false, expected one value; leave one of "
+      "the two out\n";
+  EXPECT_EQ(mesh({"--set", "certify=false", "--set", "stage1.rho=3", "--set", "certify=true"}).err, expected);
+  EXPECT_EQ(run_deliso({"explain", "-o", "x.html", "--set", "certify=false", "--set", "certify=true"}).err, expected);
+  EXPECT_TRUE(is_of_the_volume(mesh({"--set", "stage1.rho=3", "--set", "stage1.rho=3.0"})));
+}
+
+// What a file says is there to be replaced.
+TEST(StatedOptions, OptionsAndAssignmentsReplaceWhatAFileSays) {
+  const TemporaryFolder folder;
+  write_file(folder / "p.json", R"({"field": {"label": 3}, "boundary": "closed"})");
+  const ProgramResult taken = mesh({"--config", folder / "p.json", "--label", "5", "--set", "boundary=open"});
+  EXPECT_TRUE(is_of_the_volume(taken)) << taken.err;
+}
+
+TEST(StatedOptions, LengthsOfTheWorldAreComparedInVoxels) {
+  const TemporaryFolder folder;
+  std::string bytes =
+      "NRRD0005\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\nspace dimension: 3\n"
+      "space units: \"mm\" \"mm\" \"mm\"\nspace directions: (0.1,0,0) (0,0.1,0) (0,0,0.1)\nspace origin: (0,0,0)\n\n";
+  bytes += std::string(32, '\0') + std::string(32, '\1');
+  write_file(folder / "v.nrrd", bytes);
+  const auto exit_code = [&](const std::string& assignment) {
+    return run_deliso({"mesh", folder / "v.nrrd", "--isovalue", "0.5", "-o", folder / "m.ply", "--max-edge", "0.3mm",
+                       "--set", assignment})
+        .exit_code;
+  };
+  EXPECT_EQ(exit_code("size.max_edge=3"), 0);
+  EXPECT_EQ(exit_code("size.max_edge=0.3w"), 0);
+  EXPECT_EQ(exit_code("size.max_edge=0.3"), 2);
+  EXPECT_EQ(exit_code("size.max_edge=0.2mm"), 2);
+}
+
+}  // namespace
+}  // namespace deliso::testing
