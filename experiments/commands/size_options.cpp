@@ -31,7 +31,7 @@ double positive_length(const std::string& text, const std::string& option, const
 // With the checks of the parameter that the option sets; what is wrong is said of the option.
 void set_number(const std::string& text, const std::string& option, std::string_view key, Parameters& parameters) {
   if (text.empty()) return;
-  set_parameter(key, parse_json(text, option), option, parameters);
+  set_parameter(key, typed_value(text), option, parameters);
 }
 
 // "50", "area:2.5", "volume:10mm3": vertices, or a measure in voxels to its power, or in units of the world.

@@ -75,6 +75,23 @@ TEST(StatedOptions, AssignmentsThatDisagreeAreRefused) {
   EXPECT_TRUE(is_of_the_volume(mesh({"--set", "stage1.rho=3", "--set", "stage1.rho=3.0"})));
 }
 
+TEST(StatedOptions, AnOptionTakesTheNumbersThatSetTakes) {
+  for (const std::string number : {"+5", ".5e1", "5.", "5"}) {
+    const ProgramResult taken = mesh({"--max-aspect", number, "--set", "size.max_aspect=" + number});
+    EXPECT_TRUE(is_of_the_volume(taken)) << taken.err;
+  }
+  const auto expect_refused = [](const std::string& option, const std::string& expected) {
+    for (const std::string text : {"inf", "-inf", "nan", "1e999", "some", "3,5"}) {
+      EXPECT_EQ(mesh({option, text}).err, "deliso: " + option + ": " + expected + " or null, found \"" + text + "\"\n");
+    }
+  };
+  const std::string large = " and <= 9007199254740992";
+  expect_refused("--max-aspect", "size.max_aspect must be a number >= 3");
+  expect_refused("--min-angle", "size.min_angle must be a number > 0 and <= 35");
+  expect_refused("--target-vertices", "size.target_vertices must be an integer >= 4" + large);
+  expect_refused("--keep-largest", "components.keep_largest must be an integer >= 1" + large);
+}
+
 // What a file says is there to be replaced.
 TEST(StatedOptions, OptionsAndAssignmentsReplaceWhatAFileSays) {
   const TemporaryFolder folder;
