@@ -1,7 +1,6 @@
 #include "experiments/commands/stated_options.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -51,13 +50,6 @@ void append_options(const StatedOptions& stated, const Parameters& parameters, s
     add_value("--region", sizes.region, key);
 }
 
-// Lengths of the world are what they are but for the rounding of a product.
-bool are_equal(const ParameterValue& a, const ParameterValue& b) {
-  constexpr double kRounding = 1e-12;
-  const auto *x = std::get_if<double>(&a), *y = std::get_if<double>(&b);
-  return x != nullptr && y != nullptr ? std::abs(*x - *y) <= kRounding * std::abs(*x) : a == b;
-}
-
 bool is_in_world_units(std::string_view text) {
   const std::size_t end = text.find_last_not_of("23");
   return end != std::string_view::npos && (text[end] == 'w' || text.substr(0, end + 1).ends_with("mm"));
@@ -79,7 +71,7 @@ void check_agreement(const StatedOptions& stated, const Volume* volume, const Pa
     const Statement& later = statements[i];
     for (std::size_t j = 0; j < i; ++j) {
       const Statement& earlier = statements[j];
-      if (earlier.key != later.key || are_equal(earlier.value, later.value)) continue;
+      if (earlier.key != later.key || earlier.value == later.value) continue;
       throw InputError(later.text + ": states another " + std::string(later.key) + " than " + earlier.text +
                        ", expected one value; leave one of the two out");
     }

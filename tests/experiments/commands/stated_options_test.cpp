@@ -1,10 +1,12 @@
 // An option and --set that state one parameter, and two of --set.
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "experiments/config/json.h"
 #include "tests/support/program_runner.h"
 
 namespace deliso::testing {
@@ -100,22 +102,53 @@ TEST(StatedOptions, OptionsAndAssignmentsReplaceWhatAFileSays) {
   EXPECT_TRUE(is_of_the_volume(taken)) << taken.err;
 }
 
-TEST(StatedOptions, LengthsOfTheWorldAreComparedInVoxels) {
-  const TemporaryFolder folder;
-  std::string bytes =
-      "NRRD0005\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\nspace dimension: 3\n"
-      "space units: \"mm\" \"mm\" \"mm\"\nspace directions: (0.1,0,0) (0,0.1,0) (0,0,0.1)\nspace origin: (0,0,0)\n\n";
-  bytes += std::string(32, '\0') + std::string(32, '\1');
-  write_file(folder / "v.nrrd", bytes);
-  const auto exit_code = [&](const std::string& assignment) {
-    return run_deliso({"mesh", folder / "v.nrrd", "--isovalue", "0.5", "-o", folder / "m.ply", "--max-edge", "0.3mm",
-                       "--set", assignment})
-        .exit_code;
-  };
-  EXPECT_EQ(exit_code("size.max_edge=3"), 0);
-  EXPECT_EQ(exit_code("size.max_edge=0.3w"), 0);
-  EXPECT_EQ(exit_code("size.max_edge=0.3"), 2);
-  EXPECT_EQ(exit_code("size.max_edge=0.2mm"), 2);
+// Samples 0.57 mm apart, of a ball.
+class StatedLengths : public ::testing::Test {
+ protected:
+  StatedLengths() {
+    std::string bytes =
+        "NRRD0005\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nencoding: raw\nspace dimension: 3\n"
+        "space units: \"mm\" \"mm\" \"mm\"\nspace directions: (0.57,0,0) (0,0.57,0) (0,0,0.57)\n"
+        "space origin: (0,0,0)\n\n";
+    for (int k = 0; k < 8; ++k) {
+      for (int j = 0; j < 8; ++j) {
+        for (int i = 0; i < 8; ++i)
+          bytes += static_cast<char>(std::lround(200 - 40 * std::hypot(i - 3.4, j - 3.6, k - 3.3)));
+      }
+    }
+    write_file(folder_ / "v.nrrd", bytes);
+  }
+  ProgramResult mesh(const Arguments& more) {
+    Arguments arguments = {"mesh", folder_ / "v.nrrd", "--isovalue", "99.5",
+                           "-o",   folder_ / "m.ply",  "--report",   folder_ / "r.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_deliso(arguments);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(StatedLengths, AreComparedInVoxels) {
+  for (const auto& [value, exit_code] :
+       {std::pair<std::string, int>{"0.15", 0}, {"0.0855w", 0}, {"0.0855", 2}, {"0.0856mm", 2}}) {
+    const ProgramResult result = mesh({"--max-error", "0.0855mm", "--set", "size.max_error=" + value});
+    EXPECT_EQ(result.exit_code, exit_code) << value << ": " << result.err;
+  }
+}
+
+// Not 0.15000000000000002, which is the quotient of the two rounded numbers.
+TEST_F(StatedLengths, AreReportedAsStated) {
+  for (const Arguments& stated : {Arguments{"--max-error", "0.0855mm"}, {"--set", "promise.max_distance=0.0855w"}}) {
+    ASSERT_EQ(mesh(stated).exit_code, 0);
+    const Json report = Json::parse(read_file(folder_ / "r.json"));
+    EXPECT_EQ(report["promised_distance_voxels"], 0.15);
+  }
+}
+
+TEST_F(StatedLengths, ThatNoDoubleHoldsInVoxelsAreRefused) {
+  const ProgramResult refused = mesh({"--max-error", "1.7e308mm"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("--max-error: expected a finite number"), std::string::npos) << refused.err;
 }
 
 }  // namespace
