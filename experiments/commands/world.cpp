@@ -141,7 +141,7 @@ double parse_length(const std::string& text, const std::string& option, const Vo
   if (!in_millimetres && !in_world) return parse_number(text, option, text, expected);
   const std::string number = text.substr(0, text.size() - (in_millimetres ? 2 : 1));
   const double length = parse_number(number, option, text, expected);
-  if (volume == nullptr) return length;
+  if (volume == nullptr) return length > 0 ? 1 : length < 0 ? -1 : 0;
   const Vec3& s = volume->grid.spacing();
   const double unit = in_millimetres ? millimetre_of(*volume, option) : 1;
   const double voxels = without_rounding(length * unit / std::min({s.x, s.y, s.z}));

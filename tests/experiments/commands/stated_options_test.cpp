@@ -145,6 +145,26 @@ TEST_F(StatedLengths, AreReportedAsStated) {
   }
 }
 
+// Whether they are long enough is known with the volume.
+TEST_F(StatedLengths, ThatAreTooShortInVoxelsAreRefused) {
+  const std::string edge = "deliso: --max-edge: expected a length of 0.001 voxels or more, found '";
+  EXPECT_EQ(mesh({"--max-edge", "5e-324"}).err, edge + "5e-324', which is 5e-324 voxels\n");
+  EXPECT_EQ(mesh({"--max-edge", "0.000057mm"}).err, edge + "0.000057mm', which is 1e-04 voxels\n");
+  EXPECT_EQ(mesh({"--set", "size.max_edge=1e-4"}).err,
+            "deliso: --set size.max_edge=1e-4: size.max_edge must be a number >= 0.001 or null, found 0.0001\n");
+  std::string bytes = read_file(folder_ / "v.nrrd");
+  for (std::size_t at = bytes.find("0.57"); at != std::string::npos; at = bytes.find("0.57"))
+    bytes.replace(at, 4, "1e-9");
+  write_file(folder_ / "v.nrrd", bytes);
+  for (const Arguments& stated : {Arguments{"--max-edge", "1e-9mm"},
+                                  {"--max-error", "1e-9mm"},
+                                  {"--set", "size.max_edge=1e-9w"},
+                                  {"--set", "promise.max_distance=1e-9mm"}}) {
+    const ProgramResult taken = mesh(stated);
+    EXPECT_EQ(taken.exit_code, 0) << taken.err;
+  }
+}
+
 TEST_F(StatedLengths, ThatNoDoubleHoldsInVoxelsAreRefused) {
   const ProgramResult refused = mesh({"--max-error", "1.7e308mm"});
   EXPECT_EQ(refused.exit_code, 2);
