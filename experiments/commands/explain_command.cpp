@@ -13,6 +13,7 @@
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/field_options.h"
+#include "experiments/commands/stated_options.h"
 #include "experiments/config/config.h"
 #include "experiments/lesson/lesson_experiments.h"
 #include "experiments/lesson/lesson_figure.h"
@@ -51,6 +52,7 @@ MeshingOptions meshing_options(const ExplainCommandOptions& options) {
   MeshingOptions meshing;
   if (!options.config.empty()) meshing.parameters = read_parameters(options.config);
   for (const std::string& assignment : options.assignments) set_parameter(assignment, meshing.parameters);
+  check_agreement({options.assignments, {}, {}}, nullptr, meshing.parameters);
   meshing.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
   meshing.threads = parse_threads(options.threads);
   meshing.stop = &catch_stop_signals();

@@ -146,8 +146,8 @@ void check_field_options(const FieldOptions& options) {
 }
 
 void apply_field_options(const FieldOptions& options, const Volume* volume, FieldParameters& parameters) {
-  if (const std::vector<std::int32_t> labels = parse_labels(options.label); labels.size() == 1) {
-    parameters.label = labels.front();
+  if (const std::vector<std::int32_t> labels = parse_labels(options.label); !labels.empty()) {
+    parameters.label = labels.size() == 1 ? std::optional(labels.front()) : std::nullopt;
   }
   if (options.invert) parameters.invert = true;
   if (options.smooth.empty()) return;

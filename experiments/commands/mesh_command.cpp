@@ -20,6 +20,7 @@
 #include "experiments/commands/mesh_output.h"
 #include "experiments/commands/mesh_summary.h"
 #include "experiments/commands/size_options.h"
+#include "experiments/commands/stated_options.h"
 #include "experiments/commands/world.h"
 #include "experiments/config/config.h"
 #include "experiments/runs/record.h"
@@ -65,6 +66,7 @@ Parameters resolved_parameters(const MeshCommandOptions& options, const Volume* 
   if (options.closed) parameters.boundary = Boundary::kClosed;
   apply_field_options(options.field, volume, parameters.field);
   apply_size_options(options.sizes, volume, parameters);
+  check_agreement({options.assignments, options.field, options.sizes, options.closed}, volume, parameters);
   return parameters;
 }
 

@@ -1,9 +1,7 @@
 // deliso run: an experiment from a JSON file.
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "delaunay/base/check.h"
@@ -82,9 +80,7 @@ fs::path data_folder(const RunCommandOptions& options) {
 
 // The experiment's file may be the folder's own, which stays as it is, but nothing that takes its place.
 void check_experiment_stays(const RunCommandOptions& options, const Experiment& experiment, const fs::path& folder) {
-  std::vector<NamedFile> outputs;
-  outputs.reserve(outputs.size() + std::size(kResultFiles));
-  for (const std::string_view name : kResultFiles) outputs.push_back({"--out", folder / name});
+  std::vector<NamedFile> outputs = result_files(experiment, "--out", folder);
   if (read_text(options.experiment) != json_text(experiment_to_json(experiment)))
     outputs.push_back({"--out", folder / "experiment.json"});
   check_distinct({{"EXPERIMENT", options.experiment}}, outputs);

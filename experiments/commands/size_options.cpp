@@ -22,16 +22,19 @@
 namespace deliso {
 namespace {
 
-double positive_length(const std::string& text, const std::string& option, const Volume* volume) {
+double length_of_at_least(double least, const std::string& text, const std::string& option, const Volume* volume) {
   const double length = parse_length(text, option, volume);
-  if (length > 0) return length;
-  throw InputError(option + ": expected a length > 0, in voxels or like 0.5mm, found '" + text + "'");
+  if (!(length > 0))
+    throw InputError(option + ": expected a length > 0, in voxels or like 0.5mm, found '" + text + "'");
+  if (length >= least) return length;
+  throw InputError(option + ": expected a length of " + shortest_text(least) + " voxels or more, found '" + text +
+                   "', which is " + shortest_text(length) + " voxels");
 }
 
 // With the checks of the parameter that the option sets; what is wrong is said of the option.
 void set_number(const std::string& text, const std::string& option, std::string_view key, Parameters& parameters) {
   if (text.empty()) return;
-  set_parameter(key, parse_json(text, option), option, parameters);
+  set_parameter(key, typed_value(text), option, parameters);
 }
 
 // "50", "area:2.5", "volume:10mm3": vertices, or a measure in voxels to its power, or in units of the world.
@@ -99,13 +102,11 @@ void add_size_options(Command& command, SizeOptions& options) {
 
 void apply_size_options(const SizeOptions& options, const Volume* volume, Parameters& parameters) {
   if (!options.max_error.empty()) {
-    parameters.size.max_error = positive_length(options.max_error, "--max-error", volume);
-    if (*parameters.size.max_error < kLeastDistance) {
-      throw InputError("--max-error: expected a length of 1e-6 voxels or more, found '" + options.max_error +
-                       "', which is " + shortest_text(*parameters.size.max_error) + " voxels");
-    }
+    parameters.size.max_error = length_of_at_least(kLeastDistance, options.max_error, "--max-error", volume);
   }
-  if (!options.max_edge.empty()) parameters.size.max_edge = positive_length(options.max_edge, "--max-edge", volume);
+  if (!options.max_edge.empty()) {
+    parameters.size.max_edge = length_of_at_least(kLeastMaxEdge, options.max_edge, "--max-edge", volume);
+  }
   set_number(options.min_angle, "--min-angle", "size.min_angle", parameters);
   set_number(options.max_aspect, "--max-aspect", "size.max_aspect", parameters);
   set_number(options.target_vertices, "--target-vertices", "size.target_vertices", parameters);

@@ -1,10 +1,8 @@
 // deliso table: tables and plots from the records of an experiment.
 #include <algorithm>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "delaunay/base/check.h"
@@ -27,6 +25,11 @@ struct TableCommandOptions {
   bool answers = false;
 };
 
+void check_experiment_stays(const TableCommandOptions& options, const Experiment& experiment,
+                            const std::filesystem::path& target) {
+  check_distinct({{"--experiment", options.experiment}}, result_files(experiment, "-o", target));
+}
+
 // Records of several programs, which need not be of the same experiment: the words and metrics are those of the first.
 ExitCode run_comparison(const TableCommandOptions& options, const std::vector<std::filesystem::path>& folders,
                         const std::filesystem::path& target) {
@@ -36,6 +39,7 @@ ExitCode run_comparison(const TableCommandOptions& options, const std::vector<st
   if (options.answers) throw InputError("--answers: a comparison has none; leave out --by or --answers");
   const Experiment experiment =
       options.experiment.empty() ? experiment_of({folders.front()}) : read_experiment(options.experiment);
+  check_experiment_stays(options, experiment, target);
   std::cout << write_comparison(experiment, folders, target, options.by);
   return ExitCode::kDone;
 }
@@ -43,13 +47,10 @@ ExitCode run_comparison(const TableCommandOptions& options, const std::vector<st
 ExitCode run_table(const TableCommandOptions& options) {
   const std::vector<std::filesystem::path> folders(options.folders.begin(), options.folders.end());
   const std::filesystem::path target = options.output.empty() ? folders.front() : std::filesystem::path(options.output);
-  std::vector<NamedFile> outputs;
-  outputs.reserve(outputs.size() + std::size(kResultFiles));
-  for (const std::string_view name : kResultFiles) outputs.push_back({"-o", target / name});
-  check_distinct({{"--experiment", options.experiment}}, outputs);
   if (!options.by.empty()) return run_comparison(options, folders, target);
   Experiment experiment = experiment_of(folders);
   if (!options.experiment.empty()) experiment = experiment_for_records(options.experiment, experiment);
+  check_experiment_stays(options, experiment, target);
   std::vector<std::string> notes;
   const PrintedTable printed = write_tables(experiment, folders, target, options.answers, notes);
   std::cout << printed.markdown;

@@ -76,6 +76,17 @@ double millimetre_of(const Volume& volume, const std::string& option) {
                    "voxels, as in 0.5");
 }
 
+// A stated length and a spacing are decimals, each rounded to a double: what their quotient has behind 15 digits comes
+// of that, and 0.0855 mm of 0.57 mm are 0.15.
+double without_rounding(double quotient) {
+  constexpr int kDigits = 15;
+  std::array<char, 32> text{};
+  char* const end = text.data() + text.size();
+  std::from_chars(text.data(), std::to_chars(text.data(), end, quotient, std::chars_format::general, kDigits).ptr,
+                  quotient);
+  return quotient;
+}
+
 bool is_in_millimetres(std::string_view text) {
   return text.ends_with("mm") || text.ends_with("mm2") || text.ends_with("mm3");
 }
@@ -130,10 +141,12 @@ double parse_length(const std::string& text, const std::string& option, const Vo
   if (!in_millimetres && !in_world) return parse_number(text, option, text, expected);
   const std::string number = text.substr(0, text.size() - (in_millimetres ? 2 : 1));
   const double length = parse_number(number, option, text, expected);
-  if (volume == nullptr) return length;
+  if (volume == nullptr) return length > 0 ? 1 : length < 0 ? -1 : 0;
   const Vec3& s = volume->grid.spacing();
   const double unit = in_millimetres ? millimetre_of(*volume, option) : 1;
-  return length * unit / std::min({s.x, s.y, s.z});
+  const double voxels = without_rounding(length * unit / std::min({s.x, s.y, s.z}));
+  if (!std::isfinite(voxels)) throw InputError(option + ": expected " + expected + ", found '" + text + "'");
+  return voxels;
 }
 
 std::string with_length_in_voxels(const std::string& assignment, const Volume* volume) {

@@ -37,7 +37,7 @@ void check_space(const std::string& space);
 
 // A length as typed, in voxels (smallest spacings): a plain number, or with the suffix `w` in units of the world, or
 // with `mm`. Throws InputError naming the option, also where the volume's units have a name that is not known. Without
-// a volume only the form is checked.
+// a volume only form and sign of a length of the world are known: it counts as 1 voxel, 0 or -1.
 double parse_length(const std::string& text, const std::string& option, const Volume* volume);
 // An assignment `key=value` of --set with its value in voxels, where the key is a length and the value is in units of
 // the world; any other as it is.

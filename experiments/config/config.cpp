@@ -148,16 +148,17 @@ std::optional<Json> number_of_option(std::string_view text) {
 
 }  // namespace
 
+Json typed_value(const std::string& text) {
+  Json value = Json::parse(text, nullptr, false);
+  return value.is_discarded() ? number_of_option(text).value_or(Json(text)) : value;
+}
+
 void set_parameter(std::string_view assignment, Parameters& parameters) {
   const std::string source = "--set " + std::string(assignment);
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos || equals == 0) throw InputError(source + ": expected key.path=value");
   const std::string_view path = assignment.substr(0, equals);
-  const std::string text(assignment.substr(equals + 1));
-  // Text that is not JSON is taken as a string, so that a choice needs no quotes.
-  Json value = Json::parse(text, nullptr, false);
-  if (value.is_discarded()) value = number_of_option(text).value_or(Json(text));
-  set_parameter(path, value, source, parameters);
+  set_parameter(path, typed_value(std::string(assignment.substr(equals + 1))), source, parameters);
 }
 
 void set_parameter(std::string_view path, const Json& value, const std::string& source, Parameters& parameters) {

@@ -30,6 +30,10 @@ Json value_to_json(const ParameterValue& value);
 // Every parameter, also those that have their default.
 Json parameters_to_json(const Parameters& parameters);
 
+// A value as it is typed on a command line: as in JSON, but numbers like .5 and +2, too. All else is text, so that a
+// choice needs no quotes.
+Json typed_value(const std::string& text);
+
 // One `--set key.path=value`. The value is written as in JSON; the quotes of a choice may be left out. Throws
 // InputError like apply_parameters, and when the '=' is missing.
 void set_parameter(std::string_view assignment, Parameters& parameters);

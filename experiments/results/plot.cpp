@@ -182,12 +182,14 @@ class PlotMaker {
 
 }  // namespace
 
+std::string svg_name(const Plot& plot) { return plot.name + ".svg"; }
+
 std::vector<PlotFile> draw_plots(const Experiment& experiment, const Table& table, const std::vector<Json>& records) {
   const PlotMaker maker(experiment, table, records);
   std::vector<PlotFile> files;
   for (const Plot& plot : experiment.plots) {
     std::optional<std::string> svg = maker.draw(plot);
-    if (svg) files.push_back({plot.name + ".svg", std::move(*svg)});
+    if (svg) files.push_back({svg_name(plot), std::move(*svg)});
   }
   return files;
 }

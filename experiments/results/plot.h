@@ -15,6 +15,9 @@ struct PlotFile {
   std::string svg;
 };
 
+// The name of a plot's file.
+std::string svg_name(const Plot& plot);
+
 // The plots for which there is a figure at hand, in the experiment's order. `table` and `records` are the experiment's.
 std::vector<PlotFile> draw_plots(const Experiment& experiment, const Table& table, const std::vector<Json>& records);
 

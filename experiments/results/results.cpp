@@ -1,5 +1,7 @@
 #include "experiments/results/results.h"
 
+#include <array>
+#include <string_view>
 #include <system_error>
 
 #include "delaunay/base/check.h"
@@ -25,6 +27,17 @@ void make_target(const fs::path& target) {
 }
 
 }  // namespace
+
+std::vector<NamedFile> result_files(const Experiment& experiment, const std::string& option, const fs::path& folder) {
+  constexpr std::array<std::string_view, 9> kNames{"table.md",       "table.csv",       "table.json",
+                                                   "table.tex",      "table.py",        "comparison.md",
+                                                   "comparison.csv", "comparison.json", "comparison.tex"};
+  std::vector<NamedFile> files;
+  files.reserve(kNames.size() + experiment.plots.size());
+  for (const std::string_view name : kNames) files.push_back({option, folder / name});
+  for (const Plot& plot : experiment.plots) files.push_back({option, folder / svg_name(plot)});
+  return files;
+}
 
 Experiment experiment_of(const std::vector<fs::path>& folders) {
   const fs::path first = folders.front() / "experiment.json";

@@ -1,20 +1,19 @@
 // The results of an experiment in folders: records in, tables out.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "experiments/runs/experiment.h"
+#include "experiments/system/output_names.h"
 
 namespace deliso {
 
-// What write_tables and write_comparison write besides plots: no input may lie there.
-inline constexpr std::array<std::string_view, 9> kResultFiles{"table.md",       "table.csv",       "table.json",
-                                                              "table.tex",      "table.py",        "comparison.md",
-                                                              "comparison.csv", "comparison.json", "comparison.tex"};
+// What write_tables and write_comparison may write into a folder, plots included, by the option that names the folder:
+// no input may lie there.
+std::vector<NamedFile> result_files(const Experiment& experiment, const std::string& option,
+                                    const std::filesystem::path& folder);
 
 // The experiment of which these folders hold records. Throws InputError when a folder has no experiment.json, or
 // another experiment's.

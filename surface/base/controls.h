@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -52,10 +53,14 @@ class Controls {
   }
   // The same between larger pieces of work without insertions: checks the clock and the stop flag.
   bool poll() { return stopped_ || (is_over() && stop()); }
-  // Whether the next poll would say so. For several threads at once, while none polls.
+  // Whether the next poll would say so; once true, it stays true, also of all parts, however the caller's flag changes.
+  // For several threads at once, while none polls.
   [[nodiscard]] bool is_over() const {
-    return stopped_ || (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) ||
-           (budget_.seconds && watch_.seconds() > *budget_.seconds);
+    if (stopped_ || was_over_->load(std::memory_order_relaxed)) return true;
+    const bool is_over = (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) ||
+                         (budget_.seconds && watch_.seconds() > *budget_.seconds);
+    if (is_over) was_over_->store(true, std::memory_order_relaxed);
+    return is_over;
   }
   void report(std::string_view stage, std::size_t vertices, std::size_t queued) const {
     if (progress_) progress_({stage, static_cast<std::int64_t>(vertices), static_cast<std::int64_t>(queued)});
@@ -92,6 +97,8 @@ class Controls {
 
   BudgetParameters budget_;
   const std::atomic<bool>* stop_;
+  // Work that a check has left out is not known from an empty finding: whoever asks later must hear the same answer.
+  std::shared_ptr<std::atomic<bool>> was_over_ = std::make_shared<std::atomic<bool>>(false);
   std::function<void(const Progress&)> progress_;
   Observer* observer_ = nullptr;
   Stopwatch watch_;

@@ -122,6 +122,7 @@ constexpr ParameterRange kAny{};
 constexpr ParameterRange kPositive{0, true};
 constexpr ParameterRange kNotNegative{0, false};
 constexpr ParameterRange kDistance{kLeastDistance, false};
+constexpr ParameterRange kEdge{kLeastMaxEdge, false};
 constexpr ParameterRange kAtLeastOne{1, false};
 constexpr ParameterRange kAtLeastThree{3, false};
 constexpr ParameterRange kAtLeastFour{4, false};
@@ -234,7 +235,7 @@ constexpr std::array kTable = {
                                               "mesh and isosurface are within this of each other: promised in place of "
                                               "promise.max_distance; the mesh gets as "
                                               "few vertices as that allows, without criteria 1 and 2 of stage 2"),
-    row<&P::size, &SizeParameters::max_edge>("size.max_edge", kPositive, "voxels", "no edge is longer, if possible"),
+    row<&P::size, &SizeParameters::max_edge>("size.max_edge", kEdge, "voxels", "no edge is longer, if possible"),
     row<&P::size, &SizeParameters::min_angle>("size.min_angle", kAngle, "degrees",
                                               "no angle is smaller, as far as that can be: sets both rho and "
                                               "shape.min_angle"),

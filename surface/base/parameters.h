@@ -71,7 +71,7 @@ struct SizeParameters {
   // Mesh and isosurface are within this of each other, in smallest spacings; > 0. It is promised, and takes the place
   // of criteria 1 and 2, and the mesh gets as few vertices as that allows.
   std::optional<double> max_error;
-  std::optional<double> max_edge;    // no longer edge, in smallest spacings; > 0
+  std::optional<double> max_edge;    // no longer edge, in smallest spacings; >= kLeastMaxEdge
   std::optional<double> min_angle;   // no smaller angle, in degrees; > 0, <= 35: sets rho and shape.min_angle
   std::optional<double> max_aspect;  // no larger longest edge over smallest height; >= 3
   std::optional<std::int64_t> target_vertices;  // so many vertices, within 2 %; >= 4
@@ -132,6 +132,10 @@ void check_parameters(const Parameters& parameters);
 
 // The least distance that can be promised, in voxels: for less a mesh of a few cells has millions of vertices.
 inline constexpr double kLeastDistance = 1e-6;
+
+// The shortest edge that all can be asked to keep to, in voxels: for less a mesh of a few cells has millions of
+// vertices.
+inline constexpr double kLeastMaxEdge = 1e-3;
 
 // The region as the grid takes it.
 SampleRegion region_of(const RegionParameters& region);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "delaunay/triangle_contact.h"
@@ -13,6 +14,7 @@ inline bool is_without_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   constexpr double kSurelyNot = 1e-20;  // squared sine of an angle
   return !(squared_sine_of_least_angle(a, b, c) > kSurelyNot) && !has_area(a, b, c);
 }
+inline bool is_without_area(const std::array<Vec3, 3>& p) { return is_without_area(p[0], p[1], p[2]); }
 
 template <class Mesh>
 std::int64_t count_without_area(const Mesh& mesh) {

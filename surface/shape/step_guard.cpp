@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "delaunay/triangle_contact.h"
+#include "surface/mesh/triangle_area.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/mesh/triangle_shape.h"
 #include "surface/shape/place_search.h"
@@ -247,9 +248,9 @@ void StepGuard::append_meeting(std::uint32_t triangle, std::vector<std::uint32_t
   near_.clear();
   patch_.append_near(patch_.box_of(triangle), near_);
   for (const std::uint32_t u : near_) {
-    if (u == triangle || !(patch_.quality(u) > 0)) continue;
-    const std::array<std::uint32_t, 3>&corners = patch_.corners(triangle), &others = patch_.corners(u);
     const std::array<Vec3, 3> points = patch_.corner_points(triangle), other_points = patch_.corner_points(u);
+    if (u == triangle || is_without_area(other_points)) continue;
+    const std::array<std::uint32_t, 3>&corners = patch_.corners(triangle), &others = patch_.corners(u);
     if (triangle_contact(corners, points, others, other_points) != TriangleContact::kNone ||
         are_folded(corners, points, others, other_points)) {
       found.push_back(u);

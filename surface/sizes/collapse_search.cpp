@@ -8,6 +8,7 @@
 
 #include "delaunay/triangle_contact.h"
 #include "surface/certificate/triangle_nearness.h"
+#include "surface/mesh/triangle_area.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/mesh/triangle_shape.h"
 #include "surface/shape/place_search.h"
@@ -262,7 +263,7 @@ bool CollapseSearch::meets_nothing() {
     near_.clear();
     mesh_.append_near(box, near_);
     for (const std::uint32_t t : near_) {
-      if (is_removed(t) || !(mesh_.quality(t) > 0)) continue;
+      if (is_removed(t) || is_without_area(mesh_.corner_points(t))) continue;
       const TriangleContact contact =
           triangle_contact(tried_.added[i], points, mesh_.corners(t), mesh_.corner_points(t));
       if (contact != TriangleContact::kNone) return false;

@@ -82,7 +82,8 @@ class CellSearch {
     const double times = near.empty() && !surface_.is_dropped.empty() ? 1 : kLeast;
     const bool is_last = times * in_mesh.diagonal() <= most_ || depth + 1 == kMostDepth;
     if (is_last || !is_partly_near) take_from(part, near);
-    if (is_last || missed_) return;
+    // One cell may take seconds, where the mesh is coarse and the distance tiny.
+    if (is_last || missed_ || surface_.is_over()) return;
     // Along its longer sides.
     const double longest = std::max({sides.x, sides.y, sides.z});
     Vec3 center = (box.low + box.high) / 2;

@@ -132,9 +132,9 @@ TEST_F(Output, TakesThePlaceOfNoDataFileOfAHeader) {
 
 // A table of an experiment is no experiment, but may have its name.
 TEST_F(Output, TakesThePlaceOfNoExperiment) {
-  const std::string experiment =
-      R"({"title":"t","datasets":[{"name":"s","field":"sphere","size":12}],"base":{"name":"d","parameters":{}},)"
-      R"("variants":[{"name":"a","extends":"d"}],"metrics":[{"name":"v","value":"vertices"}]})";
+  const std::string experiment = R"({"name":"n","title":"t","datasets":[{"name":"s","field":"sphere","size":12}],)"
+                                 R"("base":{"name":"d","parameters":{}},"variants":[{"name":"a","extends":"d"}],)"
+                                 R"("metrics":[{"name":"v","value":"vertices"}]})";
   const std::string here = folder_.path().string();
   for (const std::string name : {"table.json", "experiment.json"}) {
     const std::string file = folder_ / name;
@@ -143,6 +143,14 @@ TEST_F(Output, TakesThePlaceOfNoExperiment) {
     EXPECT_EQ(read_file(file), experiment);
   }
   expect_clash({"table", here, "--experiment", folder_ / "table.json"}, "-o", "--experiment");
+  // Nor of one with the name of its plot.
+  const std::string plot = folder_ / "p.svg",
+                    plotted = experiment.substr(0, experiment.size() - 1) +
+                              R"(,"plots":[{"name":"p","title":"P","kind":"bars","y":["v"]}]})";
+  write_file(plot, plotted);
+  expect_clash({"run", plot, "--out", here}, "--out", "EXPERIMENT");
+  expect_clash({"table", here, "--experiment", plot}, "-o", "--experiment");
+  EXPECT_EQ(read_file(plot), plotted);
   // What a run leaves there is its own file, with which another may begin.
   const std::string out = folder_ / "out";
   fs::remove(folder_ / "experiment.json");

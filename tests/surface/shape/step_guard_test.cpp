@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "delaunay/base/rng.h"
+#include "delaunay/triangle_contact.h"
 #include "tests/support/mesh_fields.h"
 
 namespace deliso {
@@ -71,6 +72,22 @@ TEST(StepGuard, TrianglesAreNotFoldedOntoOthersInThinWalls) {
     wall.patch.undo();
   }
   EXPECT_GT(accepted, 500);
+}
+
+TEST(StepGuard, TrianglesMeetThoseWhoseSineRoundsToZero) {
+  ThinWall wall;
+  Patch patch(1);
+  for (const Vec3& p : {Vec3{0, 0, 4}, Vec3{3, 0, 4}, Vec3{1, 3, 4}}) patch.add_vertex(p);
+  const Vec3 a{1, 0.5, 3.5}, b = a + Vec3{0, 1 + 0x1p-30, 1}, c = a + Vec3{0, 1 + 0x1p-29, 1 + 0x1p-30};
+  for (const Vec3& p : {a, b, c}) patch.add_vertex(p);
+  patch.add_triangle({0, 1, 2});
+  patch.add_triangle({3, 4, 5});
+  ASSERT_EQ(patch.quality(1), 0);
+  ASSERT_TRUE(has_area(a, b, c));
+  StepGuard guard(patch, {}, wall.isosurface, {}, wall.counters);
+  std::vector<std::uint32_t> found;
+  guard.append_meeting(0, found);
+  EXPECT_EQ(found, std::vector<std::uint32_t>{1});
 }
 
 }  // namespace

@@ -4,11 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
+#include "delaunay/base/stopwatch.h"
 #include "raycast/voxel_intersection.h"
 #include "surface/certificate/exact_polygonization.h"
 #include "tests/support/mesh_distance.h"
+#include "tests/support/mesh_fields.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -119,6 +124,27 @@ TEST(MissedPlaces, AreThoseOfComponentsKeptInCellsOfBoth) {
     ASSERT_TRUE(component.has_value());
     EXPECT_EQ(surface.is_dropped[*component], 0) << cell;
   }
+}
+
+// For so small a distance one cell at the boundary of the mesh takes seconds.
+TEST(MissedPlaces, EndWithinACellWhenTheRunIsToStop) {
+  const Scene scene("plane", testing::sampled({3, 3, 3}, [](const Vec3& p) { return p.x + 0.3 * p.y - 0.2 * p.z; }),
+                    1.15);
+  const SurfaceMesh mesh = exact_polygonization(scene.surface()).mesh;
+  std::atomic<bool> stop{false};
+  const Controls controls({}, &stop, {});
+  ExactSurface surface = scene.surface();
+  surface.controls = &controls;
+  const std::vector<std::uint64_t> cells = crossed_cells(surface);
+  std::thread caller([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    stop = true;
+  });
+  const Stopwatch watch;
+  static_cast<void>(missed_places(mesh, surface, 1e-8, cells));
+  EXPECT_GE(watch.seconds(), 0.05);
+  EXPECT_LT(watch.seconds(), 2);
+  caller.join();
 }
 
 }  // namespace
