@@ -56,15 +56,21 @@ void improve_by_refinement(PatchImprovement& improvement, double goal) {
   }
 }
 
-// Turns of iterated search for each of so many bad triangles of a mesh: no fewer than these, or none.
-constexpr std::size_t kFewestTurns = 60;
-constexpr std::size_t kTrianglesPerTurn = 50, kTurnsAtLeast = 400;  // of all bad triangles together
+// Turns of iterated search for all bad triangles of a mesh together, where others have been spent already: in calls for
+// a few components from finer cubes, those of the first for all of the mesh. A quarter is always left.
+std::size_t turns_left(std::size_t triangles, std::size_t spent) {
+  constexpr std::size_t kTrianglesPerTurn = 30, kTurnsAtLeast = 400;
+  const std::size_t all = triangles / kTrianglesPerTurn;
+  return kTurnsAtLeast + all - std::min(all / 4 * 3, spent);
+}
 
-int turns_of_search(std::size_t bad, std::size_t triangles) {
-  constexpr std::size_t kMostTurns = 200;
-  if (bad == 0) return 0;
-  const std::size_t turns = std::min(kMostTurns, (kTurnsAtLeast + triangles / kTrianglesPerTurn) / bad);
-  return turns < kFewestTurns ? 0 : static_cast<int>(turns);
+constexpr std::size_t kFewestTurns = 25;  // for each of them, or none
+constexpr int kMostTurns = 200;
+constexpr std::size_t kVeryWorst = 16;  // one in so many of those searched for
+
+int turns_for_each(std::size_t bad, std::size_t turns) {
+  if (bad == 0 || turns / bad < kFewestTurns) return 0;
+  return static_cast<int>(std::min(std::size_t{kMostTurns}, turns / bad));
 }
 
 // The goal that is missed by no more than `most` triangles. Masks and labels have one bad triangle in a few hundred:
@@ -122,9 +128,16 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
     if (options.rounds >= kMostDepth) improve_by_refinement(patch, below);
   });
   if (options.rounds < kMostDepth) return;
-  const std::size_t searched = std::min(bad.size(), (kTurnsAtLeast + triangles / kTrianglesPerTurn) / kFewestTurns);
-  const int turns = turns_of_search(searched, triangles);
-  if (turns > 0) improve(searched, [&](auto& patch, double below) { patch.search_on(turns, below); });
+  const std::size_t all_turns = turns_left(triangles, stats.turns);
+  const auto search = [&](std::size_t most, int turns) {
+    const std::size_t searched = std::min(bad.size(), most);
+    improve(most, [&](auto& patch, double below) { patch.search_on(turns, below); });
+    stats.turns += searched * static_cast<std::size_t>(turns);
+  };
+  const std::size_t most = all_turns / kFewestTurns;
+  search(most, turns_for_each(std::min(bad.size(), most), all_turns));
+  // The very worst, by which a mesh is judged, once more for as long as a few would be.
+  if (bad.size() > most) search(most / kVeryWorst, kMostTurns);
   if (controls.poll()) return;
   for (const std::uint32_t t : bad) left.add(mesh, t);
 }
@@ -156,7 +169,7 @@ void replace_wrong_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> w
                     if (options.rounds >= kMostDepth) improve_by_refinement(improvement, goal);
                     // The turns are shared as if the other patches had as many left.
                     const std::size_t left = plans.size() * improvement.bad_triangles(goal).size();
-                    improvement.search_on(turns_of_search(left, triangles), goal);
+                    improvement.search_on(turns_for_each(left, turns_left(triangles, 0)), goal);
                   });
 }
 
