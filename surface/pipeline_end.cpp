@@ -171,7 +171,7 @@ void Pipeline::certify(SurfaceMesh mesh) {
   std::int64_t without_area = count_without_area(mesh);
   if (without_area > 0 && !controls_.stopped() && merge_in_world(mesh)) {
     without_area = count_without_area(mesh);
-    if (parameters_.certify) last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
+    if (parameters_.certify && result_.build.bounds_a_solid) last_ = faults_of(mesh);
   }
   if (result_.shape.seconds > 0) {
     count_bad_triangles(mesh, shape_options(parameters_), options_.threads, result_.shape);
@@ -205,6 +205,7 @@ void Pipeline::certify(SurfaceMesh mesh) {
   figures.reversed_components = last_.geometry.reversed_components;
   figures.off_box_edges = static_cast<std::int64_t>(last_.geometry.off_box_edges.size());
   figures.crossing_pairs = last_.crossing.crossing_pairs;
+  figures.touching_pairs = last_.crossing.touching_pairs;
   figures.zero_area_triangles = std::max(without_area, last_.crossing.zero_area_triangles);
   figures.vertices_off = last_.geometry.vertices_off;
   figures.mesh_off = last_.geometry.mesh_off;

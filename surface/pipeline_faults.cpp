@@ -46,7 +46,7 @@ void Pipeline::look_in_world(SurfaceMesh& mesh) {
   if (!is_exact && merge_in_world(mesh)) {
     last_.geometry = check_geometry(mesh, *surface_, promise_);
   }
-  if (!is_compared() || last_.crossing.crossing_pairs > 0 || !is_exact) {
+  if (!is_compared() || last_.crossing.meeting_pairs() > 0 || !is_exact) {
     last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
   }
 }
@@ -58,11 +58,13 @@ void Pipeline::uncross_by_steps(SurfaceMesh& mesh) {
   constexpr std::int64_t kFew = 1000;
   if (!repairs(parameters_) || !improves_shape(parameters_)) return;
   for (int round = 0; round < kMostRounds && !controls_.poll(); ++round) {
-    if (last_.crossing.crossing_pairs == 0 || last_.crossing.crossing_pairs > kFew) return;
+    if (last_.crossing.meeting_pairs() == 0 || last_.crossing.meeting_pairs() > kFew) return;
     std::vector<std::uint32_t> crossing;
-    for (const TrianglePair& pair : last_.crossing.crossing) {
-      crossing.push_back(pair.first);
-      crossing.push_back(pair.second);
+    for (const auto* pairs : {&last_.crossing.crossing, &last_.crossing.touching}) {
+      for (const TrianglePair& pair : *pairs) {
+        crossing.push_back(pair.first);
+        crossing.push_back(pair.second);
+      }
     }
     std::sort(crossing.begin(), crossing.end());
     crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());

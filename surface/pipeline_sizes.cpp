@@ -80,7 +80,7 @@ void Pipeline::fit_sizes(SurfaceMesh& mesh, const RefineOptions& options) {
     improve_within_promise(mesh, missed);
     bring_decimated_near(mesh, missed);
     timed(result_.certify_stage, [&] { look_in_world(mesh); });
-    const bool crosses = last_.crossing.crossing_pairs > 0;
+    const bool crosses = last_.crossing.meeting_pairs() > 0;
     if (!is_near || (last_.geometry.missed_points.empty() && !crosses)) break;
     missed.insert(missed.end(), last_.geometry.missed_points.begin(), last_.geometry.missed_points.end());
     if (crosses) {

@@ -77,7 +77,7 @@ void print_summary(const Meshed& meshed, std::ostream& stream) {
   stream << '\n'
          << (is_proven(result.certificate) ? "proven" : "not proven") << (field.empty() ? "" : ": " + field)
          << " (a proven mesh is manifold, oriented and homeomorphic to the isosurface component by component, no "
-         << "triangles cross, its vertices lie on the isosurface, and distances both ways"
+         << "triangles cross or touch, its vertices lie on the isosurface, and distances both ways"
          << (is_measured_within_cells(meshed.meshing.parameters)
                  ? ""
                  : ", those of the isosurface at its crossings with grid edges,")

@@ -113,7 +113,7 @@ Judged judge(const VerifyCommandOptions& options, TriangleMesh mesh, const Volum
 // What the verdict is of: its bound, and what the mesh may lack. A mesh file may name a large bound, and much left out.
 std::string scope_text(const VerifyCommandOptions& options, const Promise& promise) {
   const std::string of_file = ", as the mesh file says";
-  std::string text = "distances both ways are at most " + short_text(promise.max_distance) +
+  std::string text = "distances both ways, where they are measured, are at most " + short_text(promise.max_distance) +
                      (promise.max_distance == 1 ? " voxel" : " voxels");
   if (options.max_distance.empty() && promise.max_distance != PromiseParameters().max_distance) text += of_file;
   if (promise.dropped_components > 0) {

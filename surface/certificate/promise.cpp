@@ -24,6 +24,7 @@ std::vector<std::string> broken_promises(const PromiseFigures& figures, const Pr
     broken.emplace_back("the isosurface is singular at this isovalue");
   }
   add(figures.crossing_pairs, "pair of triangles crosses", "pairs of triangles cross", "");
+  add(figures.touching_pairs, "pair of triangles touches", "pairs of triangles touch", " beyond what they share");
   add(figures.zero_area_triangles, "triangle has", "triangles have", " no area");
   const auto add_distance = [&](std::int64_t count, const char* one, const char* many, double most, const char* off,
                                 const std::optional<double>& worst) {

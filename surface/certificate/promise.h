@@ -40,6 +40,7 @@ struct PromiseFigures {
   std::int64_t off_box_edges = 0;        // boundary edges that do not lie on one face of the box
   Verdict topology = Verdict::kNotChecked;
   std::int64_t crossing_pairs = 0;       // of triangles, in the coordinates as they are written
+  std::int64_t touching_pairs = 0;       // the same, beyond corners and edges that they share
   std::int64_t zero_area_triangles = 0;  // with corners in line: they cross nothing, but fit no promise
   std::int64_t vertices_off = 0;         // farther than max_residual from the isosurface
   std::int64_t mesh_off = 0;             // places of triangles farther than max_distance from the isosurface

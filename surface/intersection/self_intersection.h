@@ -25,6 +25,8 @@ struct SelfIntersections {
   std::int64_t zero_area_triangles = 0;  // left out
   std::vector<TrianglePair> crossing;    // the first ones in order of (first, second)
   std::vector<TrianglePair> touching;    // the same
+
+  [[nodiscard]] std::int64_t meeting_pairs() const { return crossing_pairs + touching_pairs; }
 };
 
 // Finds all pairs and keeps at most `keep` of each kind, the same for any number of threads. Precondition: indices in

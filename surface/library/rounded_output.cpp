@@ -66,15 +66,14 @@ void judge_rounding(const TriangleMesh& mesh, const MeshOutput& output, double p
   double moved = 0;
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
     moved = std::max(moved, distance(rounded.points[v], mesh.points[v]) / output.voxel());
-  const std::int64_t crossing = found.crossing_pairs;
-  const bool crosses = crossing > 0 && crossing > self_intersections(mesh).crossing_pairs;
+  const std::int64_t meeting = found.meeting_pairs();
   const std::int64_t flat = found.zero_area_triangles;
   const bool is_flat = flat > count_without_area(mesh);
   const double allowed = kMostForRounding * std::min(Promise().max_residual, promised_distance);
-  if (together == 0 && !crosses && !is_flat && moved <= allowed) return;
+  if (together == 0 && meeting == 0 && !is_flat && moved <= allowed) return;
   const std::string what = "; here vertices move by up to " + short_text(moved) + " voxels, " +
                            counted(together, "vertex coincides with another", "vertices coincide with others") + ", " +
-                           counted(crossing, "pair of triangles crosses", "pairs of triangles cross") + " and " +
+                           counted(meeting, "pair of triangles meets", "pairs of triangles meet") + " and " +
                            counted(flat, "triangle has no area", "triangles have no area") + ".";
   certificate.broken.push_back(keeps_floats(format)
                                    ? output.name + ": " + std::string(name_of(format)) +

@@ -70,8 +70,6 @@ JsonTree checks_tree(const Verification& v) {
 
 void move_places(Verification& v, const Affine& map) {
   for (Vec3& p : v.orientation.reversed_at) p = map(p);
-  for (TrianglePair& pair : v.self_intersection.found.crossing) pair.position = map(pair.position);
-  for (TrianglePair& pair : v.self_intersection.found.touching) pair.position = map(pair.position);
   for (DistanceFigure* figure : {&v.residual.distance, &v.distance.mesh_to_isosurface, &v.distance.isosurface_to_mesh})
     figure->worst = map(figure->worst);
 }

@@ -54,8 +54,6 @@ class SharedThreads {
   std::atomic<int> parts_left_;
 };
 
-std::int64_t count_of(const SelfIntersections& found) { return found.crossing_pairs + found.touching_pairs; }
-
 void add_places(const SelfIntersections& found, std::vector<Vec3>& suspects) {
   for (const auto* pairs : {&found.crossing, &found.touching}) {
     for (const TrianglePair& pair : *pairs) suspects.push_back(pair.position);
@@ -92,9 +90,9 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     stats.search = counted.search;
     stats.restarts = counted.restarts = restarts;
     // A restart that was stopped before its end does not replace a finished result.
-    const bool is_best = restarts == 0 || (count_of(found) < fewest && !controls.stopped());
+    const bool is_best = restarts == 0 || (found.meeting_pairs() < fewest && !controls.stopped());
     if (is_best) {
-      fewest = count_of(found);
+      fewest = found.meeting_pairs();
       stats = counted;
       stats.meeting_pairs = fewest;
     }
@@ -102,7 +100,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     RefinementChange change = loop.take_back();
     if (task.options.observer != nullptr) task.options.observer->restarted();
     if (is_best) least = std::move(change);
-    if (restarts == 0 && round == Round::kSlabs) before = count_of(meeting_pairs(part.mesh, threads.count()));
+    if (restarts == 0 && round == Round::kSlabs) before = meeting_pairs(part.mesh, threads.count()).meeting_pairs();
     if (fewest <= before || restarts == kMostRestarts || controls.poll()) break;
     if (restarts + 1 == kMostRestarts) {
       clear_all_clearances(part.mesh);

@@ -198,6 +198,7 @@ PromiseFigures figures_of(const Verification& v, const DistanceCounts& counts) {
   figures.off_box_edges = v.boundary.off_box_edges;
   figures.topology = v.topology.verdict;
   figures.crossing_pairs = v.self_intersection.found.crossing_pairs;
+  figures.touching_pairs = v.self_intersection.found.touching_pairs;
   figures.zero_area_triangles = m.zero_area_triangles;
   figures.vertices_off = counts.vertices;
   figures.mesh_off = counts.mesh;
@@ -252,7 +253,7 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   begin(0.3, "triangles that cross");
   v.self_intersection.found =
       self_intersections(written.empty() ? std::span<const Vec3>(mesh.points) : written, mesh.triangles, kMostPlaces);
-  v.self_intersection.pass = v.self_intersection.found.crossing_pairs == 0;
+  v.self_intersection.pass = v.self_intersection.found.meeting_pairs() == 0;
   AssignmentFaults faults;
   begin(0.4, "components");
   {

@@ -251,7 +251,8 @@ struct MeshOptions {
 // What is known of a run. Lengths in voxels: of the smallest spacing.
 struct MeshReport {
   // All that a proven mesh promises holds: it is manifold, oriented, homeomorphic to the isosurface component by
-  // component, no triangles cross, vertices lie on the isosurface, distances both ways are at most promised_distance.
+  // component, no triangles cross or touch, vertices lie on the isosurface, distances both ways (of the isosurface at
+  // least at its crossings with grid edges) are at most promised_distance.
   bool proven = false;
   bool stopped = false;    // by a budget or the callback: the mesh is valid and not finished
   std::string verdict;     // of the topology: "homeomorphic", "different", "singular_isovalue", "not_checked"

@@ -100,13 +100,15 @@ std::vector<Vec3> float_points_around(const Vec3& p) {
 }
 
 // The mesh with its points as they are stored.
+// Numbers of single precision, in as many digits as those of double precision need: with the few that tell floats
+// apart, readers that take doubles would have other points, and triangles that cross.
 std::string ascii_bytes(const TriangleMesh& mesh, const MeshComments& comments) {
   std::string text = "solid deliso" + std::string(comments.empty() ? "" : " ") + joined(comments) + "\n";
   const auto append = [&](const char* keyword, const Vec3& p) {
     text += keyword;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       text += ' ';
-      append_number(text, static_cast<float>(p[axis]));
+      append_number(text, static_cast<double>(static_cast<float>(p[axis])));
     }
     text += '\n';
   };

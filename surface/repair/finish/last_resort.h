@@ -15,12 +15,13 @@ namespace deliso {
 // What is wrong with a mesh.
 struct MeshFaults {
   GeometryCheck geometry;
-  SelfIntersections crossing;  // of its triangles, in the world's coordinates; up to kMostPairsAtLast are listed
+  SelfIntersections
+      crossing;  // and touching, of its triangles, in the world's coordinates; up to kMostPairsAtLast are listed
   MeshTopology pieces;
   AssignmentFaults places;  // of these pieces
 
   [[nodiscard]] std::int64_t count() const {
-    return geometry.vertices_off + geometry.mesh_off + geometry.reversed_components + crossing.crossing_pairs +
+    return geometry.vertices_off + geometry.mesh_off + geometry.reversed_components + crossing.meeting_pairs() +
            static_cast<std::int64_t>(geometry.missed_points.size() + geometry.off_box_edges.size() + places.count());
   }
 };

@@ -34,6 +34,23 @@ TEST_F(KeptBound, OfWhatStlRoundsFarFromTheOrigin) {
   expect_proven(input("rounded_far.nrrd"), "0", "m.stl", {"--max-error", "0.004"});
 }
 
+// In the decimals that tell floats apart, read as doubles, three pairs of triangles crossed.
+TEST_F(KeptBound, OfAsciiStl) {
+  const std::string isovalue = "0.6376550179226826";
+  expect_proven(input("ascii_floats.nrrd"), isovalue, "m.stl", {"--ascii", "--local-origin"});
+}
+
+// Rounded to the world, vertices on the walls lie within triangles that are not theirs: both commands say so.
+TEST_F(KeptBound, IsNoneWhereTrianglesTouch) {
+  const std::string volume = input("touching_on_walls.nrrd"), written = folder_ / "m.ply";
+  const ProgramResult made = run_deliso({"mesh", volume, "--isovalue", "0.5", "--closed", "-o", written});
+  EXPECT_EQ(made.exit_code, 1);
+  EXPECT_NE(made.err.find("pairs of triangles touch beyond what they share"), std::string::npos) << made.err;
+  const ProgramResult verified = run_deliso({"verify", written, volume, "--isovalue", "0.5"});
+  EXPECT_EQ(verified.exit_code, 1);
+  EXPECT_NE(verified.out.find("pairs of triangles touch"), std::string::npos) << verified.out;
+}
+
 // Twenty-eight small components lie in cells of the five that are kept.
 TEST_F(KeptBound, InCellsThatComponentsLeftOutPassThrough) {
   expect_proven(input("cells_of_both.nrrd"), "0.55", "m.ply", {"--max-error", "0.06", "--keep-largest", "5"});

@@ -160,7 +160,8 @@ TEST_F(SizeOptionsTest, WhatIsLeftOutIsToldAndKnownToVerify) {
     EXPECT_EQ(verify({"--dropped", "0"}).exit_code, 1);
   }
   mesh({"--max-error", "0.25"});
-  EXPECT_NE(verify().out.find("(distances both ways are at most 0.25 voxels, as the mesh file says)"),
+  EXPECT_NE(verify().out.find(
+                "(distances both ways, where they are measured, are at most 0.25 voxels, as the mesh file says)"),
             std::string::npos);
   EXPECT_EQ(mesh({"--keep-largest", "1"}, "m.off").exit_code, 0);
   EXPECT_EQ(verify({}, "m.off").exit_code, 0);

@@ -29,6 +29,7 @@ TEST(Promise, HasASentenceForEachCondition) {
       [](PromiseFigures& f) { f.topology = Verdict::kDifferent; },
       [](PromiseFigures& f) { f.topology = Verdict::kSingularIsovalue; },
       [](PromiseFigures& f) { f.crossing_pairs = 1; },
+      [](PromiseFigures& f) { f.touching_pairs = 1; },
       [](PromiseFigures& f) { f.vertices_off = 1; },
       [](PromiseFigures& f) { f.mesh_off = 1; },
       [](PromiseFigures& f) { f.isosurface_off = 1; },
