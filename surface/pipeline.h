@@ -83,6 +83,7 @@ class Pipeline {
   void improve_within_promise(SurfaceMesh& mesh, std::span<const Vec3> witnesses, KnownTriangles left = {});
   [[nodiscard]] bool is_compared() const;
   void look_in_world(SurfaceMesh& mesh);
+  void separate_in_world(SurfaceMesh& mesh);
   void uncross_by_steps(SurfaceMesh& mesh);
   void find_last_faults(SurfaceMesh& mesh);
   bool merge_in_world(SurfaceMesh& mesh) const;

@@ -12,6 +12,7 @@
 #include "surface/certificate/geometry_check.h"
 #include "surface/mesh/equal_vertices.h"
 #include "surface/mesh/flat_triangles.h"
+#include "surface/mesh/vertex_separation.h"
 #include "surface/pipeline.h"
 #include "surface/repair/finish/last_resort.h"
 #include "surface/repair/lattice/cell_pieces.h"
@@ -49,6 +50,17 @@ void Pipeline::look_in_world(SurfaceMesh& mesh) {
   if (!is_compared() || last_.crossing.meeting_pairs() > 0 || !is_exact) {
     last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
   }
+}
+
+// Where vertices of different parts are written at one place, their triangles touch.
+void Pipeline::separate_in_world(SurfaceMesh& mesh) {
+  if (!repairs(parameters_) || last_.crossing.meeting_pairs() == 0) return;
+  SurfaceMesh next = mesh;
+  if (separate_equal_vertices(places_in_world(mesh, *isosurface_), isosurface_->box(), next) == 0) return;
+  MeshFaults faults = faults_of(next);
+  if (faults.count() >= last_.count()) return;
+  mesh = std::move(next);
+  last_ = std::move(faults);
 }
 
 // A few triangles may cross where pinches come side by side, or once they are rounded. Finer cubes would take the place
@@ -90,6 +102,7 @@ void Pipeline::find_last_faults(SurfaceMesh& mesh) {
     look_in_world(mesh);
     find_places(mesh, last_);
   });
+  separate_in_world(mesh);
   uncross_by_steps(mesh);
   if (!repairs(parameters_) || last_.count() == 0) return;
   // With a smaller error promised, cubes that are no smaller will mostly do.
@@ -129,6 +142,7 @@ void Pipeline::find_last_faults(SurfaceMesh& mesh) {
     most = std::max(most, replaced);
   }
   result_.repair.components_polygonized += most;
+  separate_in_world(mesh);
 }
 
 // What the stage says is of the mesh that is kept, but for its time.
