@@ -51,7 +51,7 @@ struct ShapeStats : StageStats {
   std::int64_t bad_after = 0;
   std::vector<BadTriangle> worst;  // of those left, the worst first
   std::array<std::int64_t, static_cast<std::size_t>(ShapeStep::kCount)> steps{};
-  std::size_t turns = 0;           // of iterated search, as planned, over all triangles searched for
+  std::size_t turns = 0;  // of iterated search, as planned, over all triangles searched for
   SearchCounters search;
 
   // Adds the counters of steps and searches of a patch.
